@@ -3,6 +3,8 @@ add_library(seacrane_options INTERFACE)
 target_compile_features(seacrane_options INTERFACE cxx_std_20)
 # Results stay IEEE (no -ffast-math): only errno from libm is given up, which lets sqrt become one instruction.
 # -ffp-contract=off is what GCC does by itself here: a product and a sum are rounded each, on any processor.
+# Eigen would load 3-vectors two numbers at a time: after single stores a processor waits for these.
+target_compile_definitions(seacrane_options INTERFACE EIGEN_UNALIGNED_VECTORIZE=0)
 if(MSVC)  # clang-cl; not run by us
   target_compile_options(seacrane_options INTERFACE /bigobj /utf-8)
   target_compile_definitions(seacrane_options INTERFACE NOMINMAX)

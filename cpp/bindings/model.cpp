@@ -231,11 +231,14 @@ class Evaluator {
   }
   /// Factor by which terms cancel in the recursive form at a state.
   double condition(double t, const Array& y) {
-    if (!steps_recursive()) {
+    auto* const recursive = dynamic_cast<RecursiveSystem*>(&stepped());
+    if (recursive == nullptr) {
       throw std::invalid_argument("condition: belongs to an Evaluator of formulation \"recursive\"");
     }
-    evaluate(t, y);
-    return stepped().condition();
+    check(y);
+    std::vector<double> state(recursive->size());
+    bodies_.read(t, y.data(), state.data());
+    return recursive->condition(t, state.data());
   }
   py::dict time_parts(double t, const Array& y, long count) {
     check(y);

@@ -24,7 +24,7 @@ void check_mass(const HydroGroupDescription& d, const HydroGroup& group, const M
     frames[idx(group.vessels[i])] = YawFrame<double>(k);
     const auto at = static_cast<Eigen::Index>(6 * i);
     mass.block<6, 6>(at, at) = rigid_mass_matrix(model.bodies[idx(vessel.body)], k.rotation) +
-                               frames[idx(group.vessels[i])].to_inertial(vessel.added_mass);
+                               frames[idx(group.vessels[i])].inertia(vessel.added_mass).matrix();
   }
   group.couple<double>(frames.data(),
                        [&](const HydroGroup::Pair& pair, const Mat6d& between, const Vec6d&, const Vec6d&) {

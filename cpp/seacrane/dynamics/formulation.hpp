@@ -42,8 +42,6 @@ class Formulation : public System {
   virtual void load_direction(const std::vector<Vec6d>& load, double* power, double* rates) = 0;
   /// Its terms: inputs, the limit of curves and histories are set there.
   virtual Terms& terms() = 0;
-  /// Digits lost at the last derivative(): the factor by which rounding may have grown.
-  virtual double condition() const = 0;
   virtual Dependence take_dependence() = 0;
   /// Largest residual seen by project() before it corrected anything, since the last call.
   virtual double take_residual_before_projection() = 0;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "seacrane/hydro/hydro_group.hpp"
+#include "seacrane/math/spatial.hpp"
 #include "seacrane/math/spd_inverse.hpp"
 #include "seacrane/model/model.hpp"
 
@@ -45,19 +46,17 @@ struct RigidMass {
   Vec3d center_of_mass;  // from the state point, body axes
   Mat3<T> inertia;
 
-  /// Its mass matrix about the state point, eq (12), in inertial axes.
+  /// About the state point, from which `c` leads to the centre of mass, inertial axes.
+  LeverInertia<T> at(const Vec3<T>& c, const Mat3<T>& rotation) const {
+    LeverInertia<T> out = LeverInertia<T>::zero();
+    out.add(c, {mass, Symmetric3<T>::turned(rotation * inertia, rotation)});
+    return out;
+  }
+  /// Its mass matrix, eq (12).
   Mat6<T> matrix(const Mat3<T>& rotation) const {
-    Mat6<T> m = Mat6<T>::Zero();
-    m.diagonal().template head<3>().setConstant(mass);
-    m.template bottomRightCorner<3, 3>() = (rotation * inertia) * rotation.transpose();
-    if (center_of_mass.isZero(0.0)) return m;
-    const Vec3<T> c = rotation * center_of_mass.cast<T>();
-    const Mat3<T> s = skew<T>(c);
-    m.template topRightCorner<3, 3>() = -mass * s;
-    m.template bottomLeftCorner<3, 3>() = mass * s;
-    m.template bottomRightCorner<3, 3>() += (mass * c) * -c.transpose();  // -m s s = m (c.c - c c^T)
-    m.diagonal().template tail<3>().array() += mass * c.squaredNorm();
-    return m;
+    SpatialInertia<T> out = SpatialInertia<T>::zero();
+    out += at(times<T>(rotation, center_of_mass), rotation);
+    return out.matrix();
   }
 };
 
@@ -77,22 +76,24 @@ inline Mat6d shape_mass_matrix(const BodyModel& body, const Mat3d& rotation) {
 /// A body with a full mass, without what loads add to it, about its state point; of a vessel with its added
 /// mass in the yaw-following frame. Returns b.
 template <class T>
-Vec6<T> full_terms(const Model& model, const BodyModel& body, const RigidMass<T>& rigid,
-                   const BodyKinematics<T>& k, const YawFrame<T>* frames, Mat6<T>& mass) {
-  mass = rigid.matrix(k.rotation);
+Wrench<T> full_terms(const Model& model, const BodyModel& body, const RigidMass<T>& rigid,
+                     const BodyKinematics<T>& k, const YawFrame<T>* frames, SpatialInertia<T>& mass) {
   const Vec3<T>& w = k.angular_velocity;
-  const Vec3<T> angular = mass.template bottomRightCorner<3, 3>() * w;
-  Vec6<T> bias = Vec6<T>::Zero();
-  bias.template tail<3>() = cross<T>(w, angular);
-  if (!body.center_of_mass.isZero(0.0)) {
-    const Vec3<T> c = k.rotation * body.center_of_mass.cast<T>();
-    bias.template head<3>() = rigid.mass * cross<T>(w, cross<T>(w, c));
+  const Vec3<T> c = times<T>(k.rotation, rigid.center_of_mass);
+  const LeverInertia<T> own = rigid.at(c, k.rotation);
+  const Wrench<T> bias(rigid.mass * cross<T>(w, cross<T>(w, c)), cross<T>(w, own.turning * w));
+  if (body.vessel < 0) {
+    mass = SpatialInertia<T>::zero();
+    mass += own;
+    return bias;
   }
-  if (body.vessel < 0) return bias;
   const Vessel& vessel = model.vessels[idx(body.vessel)];
   const YawFrame<T>& frame = frames[body.vessel];
-  mass += frame.to_inertial(vessel.added_mass);
-  return bias + vessel.added_mass_bias(frame);
+  mass = frame.inertia(vessel.added_mass);
+  mass += own;
+  Wrench<T> out = vessel.added_mass_bias(frame);
+  out += bias;
+  return out;
 }
 
 inline Vec6d solve_inertia(const BodyInertia& inertia, const Vec6d& load) {

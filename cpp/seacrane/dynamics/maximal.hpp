@@ -60,7 +60,6 @@ class MaximalSystem final : public Formulation {
   double tension(int element) const override;
   void load_response(const std::vector<Vec6d>& load, std::vector<Vec6d>& acceleration) override;
   void load_direction(const std::vector<Vec6d>& load, double* power, double* rates) override;
-  double condition() const override { return solver_.condition(); }
   Dependence take_dependence() override { return solver_.take_dependence(); }
   double take_residual_before_projection() override;
   std::string describe(std::size_t component) const override;

@@ -91,7 +91,9 @@ void Terms::evaluate_inertia(double t, const double* memory) {
       continue;
     }
     out.full = true;
-    bias_[idx(b)] = full_terms(m, body, mass_of(body), k, frames_.data(), out.mass);
+    SpatialInertia<double> mass;
+    bias_[idx(b)] = full_terms(m, body, mass_of(body), k, frames_.data(), mass).vector();
+    out.mass = mass.matrix();
     if (!added.empty()) out.mass += added[idx(b)];
     out.inverse = spd_inverse(out.mass);
   }

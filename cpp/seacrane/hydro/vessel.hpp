@@ -90,13 +90,16 @@ struct YawFrame {
 
   T pitch_rate() const { return twist[4]; }
 
-  /// 6 x 6 in the yaw frame to inertial axes.
-  Mat6<T> to_inertial(const Mat6d& a) const { return between<T>(*this, a, *this); }
+  /// A symmetric 6 x 6 in the yaw frame to inertial axes.
+  SpatialInertia<T> inertia(const Mat6d& a) const;
 
   Vec6<T> to_inertial(const Vec6<T>& w) const {
+    const Vec3<T> force = out_of_frame({w[0], w[1], w[2]}), moment = out_of_frame({w[3], w[4], w[5]});
+    return {force[0], force[1], force[2], moment[0], moment[1], moment[2]};
+  }
+  Vec3<T> out_of_frame(const Vec3<T>& v) const {
     const T cosine = rotation(0, 0), sine = rotation(1, 0);
-    return {cosine * w[0] - sine * w[1], sine * w[0] + cosine * w[1], w[2],
-            cosine * w[3] - sine * w[4], sine * w[3] + cosine * w[4], w[5]};
+    return {cosine * v[0] - sine * v[1], sine * v[0] + cosine * v[1], v[2]};
   }
   /// Components in the yaw frame of a vector in inertial axes.
   Vec3<T> in_frame(const Vec3<T>& v) const {
@@ -111,22 +114,39 @@ struct YawFrame {
   }
 };
 
+/// Of that the 3 x 3 from (i, j) on.
+template <class T>
+Mat3<T> part_between(const YawFrame<T>& loads, const Mat6d& a, int i, int j, const YawFrame<T>& motions) {
+  const T cosine = motions.rotation(0, 0), sine = motions.rotation(1, 0);
+  Vec3<T> x, y, z;  // columns of a R^T
+  for (int k = 0; k < 3; ++k) {
+    x[k] = cosine * T(a(i + k, j)) - sine * T(a(i + k, j + 1));
+    y[k] = sine * T(a(i + k, j)) + cosine * T(a(i + k, j + 1));
+    z[k] = T(a(i + k, j + 2));
+  }
+  Mat3<T> out;
+  out.col(0) = loads.out_of_frame(x);
+  out.col(1) = loads.out_of_frame(y);
+  out.col(2) = loads.out_of_frame(z);
+  return out;
+}
+
 template <class T>
 Mat6<T> between(const YawFrame<T>& loads, const Mat6d& a, const YawFrame<T>& motions) {
-  const T cosine = motions.rotation(0, 0), sine = motions.rotation(1, 0);
   Mat6<T> out;
   for (int j = 0; j < 6; j += 3) {
-    Vec6<T> x, y, z;  // columns of a R^T
-    for (int i = 0; i < 6; ++i) {
-      x[i] = cosine * T(a(i, j)) - sine * T(a(i, j + 1));
-      y[i] = sine * T(a(i, j)) + cosine * T(a(i, j + 1));
-      z[i] = T(a(i, j + 2));
+    for (int i = 0; i < 6; i += 3) {
+      out.template block<3, 3>(i, j) = part_between(loads, a, i, j, motions);
     }
-    out.col(j) = loads.to_inertial(x);
-    out.col(j + 1) = loads.to_inertial(y);
-    out.col(j + 2) = loads.to_inertial(z);
   }
   return out;
+}
+
+template <class T>
+SpatialInertia<T> YawFrame<T>::inertia(const Mat6d& a) const {
+  return {Symmetric3<T>::lower(part_between(*this, a, 0, 0, *this)),
+          part_between(*this, a, 3, 0, *this).transpose(),
+          Symmetric3<T>::lower(part_between(*this, a, 3, 3, *this))};
 }
 
 /// Linear hydrodynamics of one vessel about its reference point (its state point).
@@ -153,9 +173,15 @@ struct Vessel {
 
   /// -R A d/dt(R^T v) = -(R A R^T) vdot - bias: bias of the added mass, inertial axes.
   template <class T>
-  Vec6<T> added_mass_bias(const YawFrame<T>& f) const {
-    const Vec6<T> in_yaw_frame = added_mass.cast<T>() * f.turning();
-    return f.to_inertial(in_yaw_frame);
+  Wrench<T> added_mass_bias(const YawFrame<T>& f) const {
+    const T surge = f.yaw_rate * f.twist[1], sway = -(f.yaw_rate * f.twist[0]);  // YawFrame::turning()
+    const T roll = f.yaw_rate * f.twist[4], pitch = -(f.yaw_rate * f.twist[3]);
+    const auto turned = [&](int i) {
+      return added_mass(i, 0) * surge + added_mass(i, 1) * sway + added_mass(i, 3) * roll +
+             added_mass(i, 4) * pitch;
+    };
+    return {f.out_of_frame({turned(0), turned(1), turned(2)}),
+            f.out_of_frame({turned(3), turned(4), turned(5)})};
   }
 
   /// Displacement (surge, sway, heave) from the mean position, in axes of the mean heading.
@@ -172,15 +198,17 @@ struct Vessel {
   template <class T>
   void apply(const LoadInput<T>& in, const YawFrame<T>& f, const T* x, T* x_rate, LoadSum<T>& out) const {
     const auto& k = in.bodies[body];
-    damp(f, out);
+    Vec6<T> load = damping(f, out);
     restore(f, k, out);
     const int fluid = fluid_states();
     if (fast) fast->rates<T>({k.velocity[0], k.velocity[1], f.yaw_rate}, x + fluid, x_rate + fluid);
     if (fluid > 0) {
       Vec6<T> mu = Vec6<T>::Zero();
       std::get<Memory>(memory).template evaluate<T>(f.twist.data(), x, x_rate, mu.data());
-      radiate(f, mu, out);
+      out.add_power(-f.twist.dot(mu));
+      load -= mu;
     }
+    add(f, load, out);
   }
 
   /// Adds the load -mu of the memory; a convolution has its own history and is evaluated by whoever keeps it.
@@ -200,8 +228,9 @@ struct Vessel {
   }
 
  private:
+  /// The load of the damping, in the yaw frame; adds its power.
   template <class T>
-  void damp(const YawFrame<T>& f, LoadSum<T>& out) const {
+  Vec6<T> damping(const YawFrame<T>& f, LoadSum<T>& out) const {
     using std::abs;
     const Vec6<T> linear = linear_damping.cast<T>() * f.twist;
     Vec6<T> quadratic;
@@ -209,10 +238,9 @@ struct Vessel {
       const T u = f.twist[i];
       quadratic[i] = T(quadratic_damping[i]) * select(u < T(0), T(-u), u) * u;
     }
-    const Vec6<T> sum = linear + quadratic;
-    const Vec6<T> load = -sum;
-    add(f, load, out);
-    out.add_power(-f.twist.dot(sum));
+    const Vec6<T> load = -(linear + quadratic);
+    out.add_power(f.twist.dot(load));
+    return load;
   }
 
   template <class T>
@@ -220,18 +248,16 @@ struct Vessel {
     const Vec3<T> angles = angles_from_mean(f), shift = displacement(k);
     const Vec3<T> eta(shift[2], angles[0], angles[1]);
     const Vec3<T> load = restoring.cast<T>() * eta;
-    const T yaw_spring = T(mooring_stiffness[2]) * angles[2];
-    const Vec3<T> moment = f.rotation * f.moment_of(load[1], load[2], yaw_spring);
+    const T yaw_damper = T(mooring_damping[2]) * f.yaw_rate;
+    const T yaw_load = T(mooring_stiffness[2]) * angles[2] + yaw_damper;
     // Springs and dampers of surge and sway act along the axes of the mean heading.
     const Mat3<T> mean = mean_axes.cast<T>();
     const Vec3<T> rate = mean.transpose() * k.velocity;
     const Vec3<T> spring(-T(mooring_stiffness[0]) * shift[0], -T(mooring_stiffness[1]) * shift[1], -load[0]);
     const Vec3<T> damper(-T(mooring_damping[0]) * rate[0], -T(mooring_damping[1]) * rate[1], T(0));
     const Vec3<T> force = mean * (spring + damper);
-    const T yaw_damper = T(mooring_damping[2]) * f.yaw_rate;
-    const Vec3<T> yaw_moment = f.rotation * f.moment_of(T(0), T(0), yaw_damper);
     out.wrench[body].force += force;
-    out.wrench[body].moment += moment + yaw_moment;
+    out.wrench[body].moment += f.out_of_frame(f.moment_of(load[1], load[2], yaw_load));
     out.add_power(damper.dot(rate) - yaw_damper * f.yaw_rate);
   }
 

@@ -35,6 +35,18 @@ struct Symmetric3 {
     return {entry(0, 0), entry(1, 0), entry(1, 1), entry(2, 0), entry(2, 1), entry(2, 2)};
   }
 
+  /// By cofactors: one division, where a factorisation waits for three.
+  [[gnu::always_inline]] Symmetric3 inverse() const {
+    const T a = yy * zz - zy * zy, b = zx * zy - yx * zz, c = yx * zy - yy * zx;
+    const T over = T(1) / (xx * a + yx * b + zx * c);
+    return {over * a,
+            over * b,
+            over * (xx * zz - zx * zx),
+            over * c,
+            over * (yx * zx - xx * zy),
+            over * (xx * yy - yx * yx)};
+  }
+
   [[gnu::always_inline]] Mat3<T> full() const {
     Mat3<T> out;
     write(out);
@@ -170,6 +182,24 @@ struct CompactInertia {
   }
 };
 
+/// Compact inertias about one point, from which levers lead to them.
+template <class T>
+struct LeverInertia {
+  T mass;
+  Vec3<T> moment;  // mass x lever
+  Symmetric3<T> turning;
+
+  static LeverInertia zero() { return {T(0), Vec3<T>::Zero(), Symmetric3<T>::zero()}; }
+  [[gnu::always_inline]] void add(const Vec3<T>& lever, const CompactInertia<T>& inertia) {
+    const Vec3<T> own = inertia.mass * lever;
+    mass += inertia.mass;
+    moment += own;
+    turning += inertia.turning;
+    turning += Symmetric3<T>::diagonal(dot<T>(own, lever));
+    turning -= Symmetric3<T>::outer(own, lever);
+  }
+};
+
 /// Symmetric, in blocks of forces and moments: wrench = inertia * acceleration.
 template <class T>
 class SpatialInertia {
@@ -178,6 +208,9 @@ class SpatialInertia {
   /// From a matrix whose lower triangle alone is read.
   explicit SpatialInertia(const Mat6<T>& m) { *this = m; }
   explicit SpatialInertia(const CompactInertia<T>& inertia) { *this = inertia; }
+  /// `coupling`: forces for turning.
+  SpatialInertia(const Symmetric3<T>& moving, const Mat3<T>& coupling, const Symmetric3<T>& turning)
+      : moving_(moving), turning_(turning), coupling_(coupling) {}
   SpatialInertia& operator=(const Mat6<T>& m) {
     moving_ = Symmetric3<T>::lower(m.template topLeftCorner<3, 3>());
     coupling_ = m.template bottomLeftCorner<3, 3>().transpose();
@@ -194,6 +227,7 @@ class SpatialInertia {
 
   const Symmetric3<T>& moving() const { return moving_; }
   const Symmetric3<T>& turning() const { return turning_; }
+  const Mat3<T>& coupling() const { return coupling_; }
   /// Whether it is known that neither forces turn it nor moments move it.
   bool is_apart() const {
     if constexpr (std::is_floating_point_v<T>) return coupling_.isZero(T(0));
@@ -235,15 +269,23 @@ class SpatialInertia {
         Symmetric3<T>{gained(0, 0), gained(1, 0), gained(1, 1), gained(2, 0), gained(2, 1), gained(2, 2)};
   }
   [[gnu::always_inline]] void add_shifted_from(const Vec3<T>& reach, const CompactInertia<T>& inertia) {
-    const T& m = inertia.mass;
-    const Vec3<T> moment = m * reach;
-    moving_ += Symmetric3<T>::diagonal(m);
-    coupling_(0, 1) += moment[2], coupling_(1, 0) -= moment[2];
-    coupling_(1, 2) += moment[0], coupling_(2, 1) -= moment[0];
-    coupling_(2, 0) += moment[1], coupling_(0, 2) -= moment[1];
-    turning_ += inertia.turning;
-    turning_ += Symmetric3<T>::diagonal(moment.dot(reach));
-    turning_ -= Symmetric3<T>::outer(moment, reach);
+    LeverInertia<T> one = LeverInertia<T>::zero();
+    one.add(reach, inertia);
+    *this += one;
+  }
+  [[gnu::always_inline]] SpatialInertia& operator+=(const LeverInertia<T>& b) {
+    moving_ += Symmetric3<T>::diagonal(b.mass);
+    coupling_(0, 1) += b.moment[2], coupling_(1, 0) -= b.moment[2];
+    coupling_(1, 2) += b.moment[0], coupling_(2, 1) -= b.moment[0];
+    coupling_(2, 0) += b.moment[1], coupling_(0, 2) -= b.moment[1];
+    turning_ += b.turning;
+    return *this;
+  }
+  SpatialInertia& operator+=(const SpatialInertia& b) {
+    moving_ += b.moving_;
+    coupling_ += b.coupling_;
+    turning_ += b.turning_;
+    return *this;
   }
   /// *this -= a b^T, or a sum of such products of which only the whole is symmetric.
   [[gnu::always_inline]] void subtract_outer(const Wrench<T>& a, const Wrench<T>& b) {

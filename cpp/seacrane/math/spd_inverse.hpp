@@ -12,7 +12,6 @@ namespace seacrane {
 template <int n, class T>
 struct SpdFactor {
   using Square = Eigen::Matrix<T, n, n>;
-  using Vector = Eigen::Matrix<T, n, 1>;
 
   Square l;  // below the diagonal L
   T over_pivot[n];
@@ -32,55 +31,44 @@ struct SpdFactor {
       for (int i = j + 1; i < n; ++i) l(i, j) *= over_pivot[j];
     }
   }
-
-  Vector solve(Vector x) const {
-#pragma GCC unroll 6
-    for (int j = 0; j < n; ++j) {
-#pragma GCC unroll 6
-      for (int i = j + 1; i < n; ++i) x[i] -= l(i, j) * x[j];
-    }
-#pragma GCC unroll 6
-    for (int j = n - 1; j >= 0; --j) {
-      x[j] *= over_pivot[j];
-#pragma GCC unroll 6
-      for (int i = j + 1; i < n; ++i) x[j] -= l(i, j) * x[i];
-    }
-    return x;
-  }
 };
 
-/// The factors of an inertia; of one whose moving and turning are apart those of either alone, which are the
-/// same numbers.
+/// An inertia M H; H^T C factored in its blocks, by one division each: M^-1, M^-1 H, and the inverse of
+/// C - H^T M^-1 H. Where moving and turning are apart, H = 0, they give the same numbers as either alone.
 template <class T>
 class InertiaFactor {
  public:
   void take(const CompactInertia<T>& inertia) {
-    take_apart(Symmetric3<T>::diagonal(inertia.mass), inertia.turning);
+    is_apart_ = true;
+    moving_ = Symmetric3<T>::diagonal(T(1) / inertia.mass);
+    turning_ = inertia.turning.inverse();
   }
   void take(const SpatialInertia<T>& inertia) {
-    if (inertia.is_apart()) return take_apart(inertia.moving(), inertia.turning());
-    is_apart_ = false;
-    whole_ = SpdFactor<6, T>(inertia.matrix());
+    is_apart_ = inertia.is_apart();
+    moving_ = inertia.moving().inverse();
+    if (is_apart_) {
+      turning_ = inertia.turning().inverse();
+      return;
+    }
+    const Mat3<T>& h = inertia.coupling();
+    for (int j = 0; j < 3; ++j) carried_.col(j) = moving_ * Vec3<T>(h.col(j));
+    const auto less = [&](int i, int j) { return dot<T>(h.col(i), carried_.col(j)); };
+    Symmetric3<T> left = inertia.turning();
+    left -= {less(0, 0), less(1, 0), less(1, 1), less(2, 0), less(2, 1), less(2, 2)};
+    turning_ = left.inverse();
   }
 
-  Vec6<T> solve(const Vec6<T>& x) const {
-    if (!is_apart_) return whole_.solve(x);
-    Vec6<T> out;
-    out.template head<3>() = moving_.solve(x.template head<3>());
-    out.template tail<3>() = turning_.solve(x.template tail<3>());
-    return out;
+  /// The acceleration under a wrench.
+  Twist<T> solve(const Wrench<T>& w) const {
+    if (is_apart_) return {moving_ * w.force(), turning_ * w.moment()};
+    const Vec3<T> turning = turning_ * Vec3<T>(w.moment() - times_transposed<T>(carried_, w.force()));
+    return {moving_ * w.force() - times<T>(carried_, turning), turning};
   }
 
  private:
-  void take_apart(const Symmetric3<T>& moving, const Symmetric3<T>& turning) {
-    is_apart_ = true;
-    moving_ = SpdFactor<3, T>(moving.full());
-    turning_ = SpdFactor<3, T>(turning.full());
-  }
-
   bool is_apart_ = true;
-  SpdFactor<3, T> moving_, turning_;
-  SpdFactor<6, T> whole_;
+  Symmetric3<T> moving_, turning_;
+  Mat3<T> carried_;  // M^-1 H
 };
 
 /// Inverse of such a matrix: L^-T D^-1 L^-1.

@@ -6,6 +6,7 @@
 #include <cstring>
 #include <utility>
 
+#include "seacrane/math/clones.hpp"
 #include "seacrane/sea/require.hpp"
 #include "seacrane/sea/sincos.hpp"
 
@@ -49,8 +50,8 @@ ExactWaveLoad::ExactWaveLoad(WaveComponents waves, const Eigen::Ref<const Eigen:
     const std::complex<double> at_vessel = std::polar(a, phase);
     Coefficients c{};
     const auto set = [&c](std::size_t channel, std::complex<double> p) {
-      c.real[channel / 2][channel % 2] = p.real();
-      c.imaginary[channel / 2][channel % 2] = p.imag();
+      c.real[channel / side][channel % side] = p.real();
+      c.imaginary[channel / side][channel % side] = p.imag();
     };
     for (std::size_t j = 0; j < 6; ++j) {
       set(j, at_vessel * transfer(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)));
@@ -102,6 +103,15 @@ ExactWaveLoad::KnotPhases::KnotPhases(const ExactWaveLoad& load, double step)
   sea::sincos_of(omega_.data(), omega_.size(), largest_omega_, step, turn_sine_.data(), turn_cosine_.data());
 }
 
+SEACRANE_CLONES("avx2")
+void ExactWaveLoad::KnotPhases::turn() {
+  for (std::size_t i = 0; i < omega_.size(); ++i) {
+    const double cosine = cosine_[i], sine = sine_[i];
+    cosine_[i] = cosine * turn_cosine_[i] - sine * turn_sine_[i];
+    sine_[i] = sine * turn_cosine_[i] + cosine * turn_sine_[i];
+  }
+}
+
 void ExactWaveLoad::KnotPhases::move_to(std::int64_t number) {
   const std::int64_t begin = number - ((number % restart) + restart) % restart;
   if (!(begin <= number_ && number_ <= number)) {
@@ -109,15 +119,10 @@ void ExactWaveLoad::KnotPhases::move_to(std::int64_t number) {
                    sine_.data(), cosine_.data());
     number_ = begin;
   }
-  for (; number_ < number; ++number_) {
-    for (std::size_t i = 0; i < omega_.size(); ++i) {
-      const double cosine = cosine_[i], sine = sine_[i];
-      cosine_[i] = cosine * turn_cosine_[i] - sine * turn_sine_[i];
-      sine_[i] = sine * turn_cosine_[i] + cosine * turn_sine_[i];
-    }
-  }
+  for (; number_ < number; ++number_) turn();
 }
 
+SEACRANE_CLONES("avx2")
 void ExactWaveLoad::evaluate(const KnotPhases& phases, double* value, double* rate,
                              double* acceleration) const {
   Sums<3> sums = {};
@@ -148,8 +153,7 @@ std::array<WaveChannels, 2> ExactWaveLoad::bounds() const {
   for (std::size_t i = 0; i < coefficients_.size(); ++i) {
     const double factor = std::pow(waves_.omega()[i], 12);
     for (std::size_t j = 0; j < wave_channels; ++j) {
-      const double size =
-          std::hypot(coefficients_[i].real[j / 2][j % 2], coefficients_[i].imaginary[j / 2][j % 2]);
+      const double size = std::abs(coefficient(i, j));
       sum[0][j] += size;
       sum[1][j] += factor * size;
     }

@@ -50,6 +50,7 @@ class ExactWaveLoad {
 
    private:
     friend class ExactWaveLoad;
+    void turn();
     std::vector<double> omega_, turn_cosine_, turn_sine_, cosine_, sine_;
     double largest_omega_, step_;
     std::int64_t number_ = std::numeric_limits<std::int64_t>::min();
@@ -61,16 +62,17 @@ class ExactWaveLoad {
   /// a X exp(i phase) of a component at the mean position, of a channel.
   std::complex<double> coefficient(std::size_t component, std::size_t channel) const {
     const Coefficients& c = coefficients_[component];
-    return {c.real[channel / 2][channel % 2], c.imaginary[channel / 2][channel % 2]};
+    return {c.real[channel / side][channel % side], c.imaginary[channel / side][channel % side]};
   }
   /// sum_i |a_i X_ij| omega_i^n per channel for n = 0 and 12: no |d^n F_j / dt^n| ever exceeds it.
   std::array<WaveChannels, 2> bounds() const;
 
  private:
   static constexpr std::size_t lanes = 8;  // channels, padded to whole packs
-  static constexpr std::size_t packs = lanes / 2;
-  // Two doubles in one register of every 64-bit processor; gcc and clang spell it alike.
-  using Pack = double __attribute__((vector_size(16)));
+  static constexpr std::size_t side = 4;   // of a pack
+  static constexpr std::size_t packs = lanes / side;
+  // One register, or two, aligned as all that new gives; gcc and clang spell it alike.
+  using Pack = double __attribute__((vector_size(side * sizeof(double)), aligned(16)));
   struct Coefficients {
     Pack real[packs], imaginary[packs];
   };

@@ -43,6 +43,9 @@ struct HermiteWeights {
   }
 };
 
+/// All channels at s, through these four knots.
+void interpolate(double s, const TableKnot* const (&knots)[4], double (&out)[TableKnot::lanes]);
+
 inline constexpr double hermite_remainder = 0.177978515625 / 479001600.0;  // 0.5625^3 / 12!
 
 template <class Source>
@@ -128,15 +131,10 @@ class KnotTable {
       sea::require(false, Source::object, "time", t, "give a finite time in s within 2^52 table steps");
     }
     const auto number = static_cast<std::int64_t>(place);
-    const HermiteWeights w((t - place * step_) * inverse_step_);
-    double sum[TableKnot::lanes] = {};
-    for (int k = 0; k < 4; ++k) {
-      const TableKnot& knot = this->knot(number + k - 1, block);
-      for (std::size_t j = 0; j < TableKnot::lanes; ++j) {
-        sum[j] +=
-            w.value[k] * knot.value[j] + w.rate[k] * knot.rate[j] + w.acceleration[k] * knot.acceleration[j];
-      }
-    }
+    const TableKnot* knots[4];
+    for (int k = 0; k < 4; ++k) knots[k] = &this->knot(number + k - 1, block);
+    double sum[TableKnot::lanes];
+    interpolate((t - place * step_) * inverse_step_, knots, sum);
     std::copy_n(sum, channels, out);
   }
 

@@ -47,8 +47,8 @@ class ArticulatedTree {
   /// Positions and speeds of given poses and twists; what leaves the joints open is dropped.
   void read(const BodyKinematics<T>* bodies, T* q, T* u) const;
 
-  /// Inertia of a body about its state point, for the next factor(); of a mass matrix of a leaf only the mass
-  /// and the inertia are read.
+  /// Inertia of a body about its state point, for the next factor(); of a leaf's only the mass and
+  /// what turns are read.
   void set_inertia(int body, const CompactInertia<T>& inertia) {
     Body& to = bodies_[idx(body)];
     if (to.leaf) {
@@ -57,12 +57,12 @@ class ArticulatedTree {
       to.inertia = inertia;
     }
   }
-  void set_inertia(int body, const Mat6<T>& mass) {
+  void set_inertia(int body, const SpatialInertia<T>& inertia) {
     Body& to = bodies_[idx(body)];
     if (to.leaf) {
-      to.compact = {mass(0, 0), Symmetric3<T>::lower(mass.template bottomRightCorner<3, 3>())};
+      to.compact = {inertia.moving().xx, inertia.turning()};
     } else {
-      to.inertia = mass;
+      to.inertia = inertia;
     }
   }
   /// Mass between the roots at two places of coupled ones, the first behind the second; it stays until it is
@@ -76,7 +76,7 @@ class ArticulatedTree {
   void factor(bool coupled = true);
   /// Takes the bodies' mass matrices, then factors.
   void factor(const Mat6<T>* mass, bool coupled = true) {
-    for (int b = 0; b < ground_; ++b) set_inertia(b, mass[b]);
+    for (int b = 0; b < ground_; ++b) set_inertia(b, SpatialInertia<T>(mass[b]));
     factor(coupled);
   }
   /// Largest factor by which inertias cancelled in the last factor(mass), like S_ii / d_i in maximal
@@ -123,7 +123,11 @@ class ArticulatedTree {
              const T* driven = nullptr) {
     for (int b = 0; b < ground_; ++b) set_load(b, Wrench<T>(load[b]));
     solve(moving, u_rate, torque, driven);
-    for (int b = 0; b <= ground_; ++b) acceleration[b] = this->acceleration(b).vector();
+    write_accelerations(acceleration);
+  }
+  /// Of the bodies at the last solve(), ground last.
+  void write_accelerations(Vec6<T>* out) const {
+    for (int b = 0; b <= ground_; ++b) out[b] = acceleration(b).vector();
   }
 
  private:
@@ -167,7 +171,7 @@ class ArticulatedTree {
   };
   /// Of a cluster.
   struct Joint {
-    // (S^T I S)^-1; of one that is driven S^T I S; of a leaf that is held, of its 3 x 3.
+    // (S^T I S)^-1; of one that is driven S^T I S.
     Mat6<T> inverse = Mat6<T>::Zero();
     // (S^T I S)^-1 (-S^T p); of one that is driven its rate and -S^T p; of one that is held, I^-1 p.
     Vec6<T> torque = Vec6<T>::Zero();
@@ -199,9 +203,6 @@ class ArticulatedTree {
   void gather_held(const Cluster& c, Joint& joint, bool moving);
   template <class Branch>
   void spread_held(const Cluster& c, Joint& joint, bool moving, T* u_rate);
-
-  /// Acceleration of a held child under a wrench alone.
-  Twist<T> response(const Body& child, const Joint& joint, const Wrench<T>& wrench) const;
 
   const std::vector<Cluster>& clusters() const { return kinematics_.tree().clusters; }
 

@@ -63,6 +63,9 @@ void make_slender(Strut& s, const TreeJoint& hinge) {
   frame.col(2) = line.cross(frame.col(1)).normalized();
   s.lower_axes *= frame;
   s.upper_axes *= frame;
+  s.lower_lever = s.lower_axes.transpose() * -s.lower_end;
+  s.upper_lever = s.upper_axes.transpose() * -s.upper_end;
+  s.alike = s.lower_axes == s.upper_axes;
   s.slender = true;
 }
 

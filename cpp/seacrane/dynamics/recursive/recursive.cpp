@@ -9,6 +9,7 @@
 #include "seacrane/dynamics/projection.hpp"
 #include "seacrane/dynamics/recursive/tree_branches.hpp"
 #include "seacrane/dynamics/state_names.hpp"
+#include "seacrane/math/clones.hpp"
 
 namespace seacrane {
 
@@ -64,6 +65,7 @@ RecursiveSystem::RecursiveSystem(std::shared_ptr<Terms> terms)
   position_rate_.assign(idx(tree_.positions), 0.0);
   inertial_speed_rates_ = MatXd::Zero(tree_.speeds, tensions_.count());
   force_response_.resize(static_cast<std::size_t>(tensions_.count()));
+  keeps_terms_ = loops_.rows() > 0;
   layout_.speeds = tree_.positions;
   layout_.memory = layout_.speeds + tree_.speeds;
   layout_.work = layout_.memory + model_.layout.work - model_.layout.memory;
@@ -123,18 +125,20 @@ void RecursiveSystem::place_as_given(const double* y) {
   articulated_.place(y, y + layout_.speeds, terms_->kinematics());
 }
 
-/// Keeps mass matrices, of compact bodies the part that turns with the body.
+/// Keeps mass matrices where they are asked for, of compact bodies the part that turns with the body.
 void RecursiveSystem::evaluate_inertia(double t, const double* y) {
   struct Kept {
-    std::vector<Mat6d>& mass;
-    void operator()(int body, const Mat6d& m) const { mass[idx(body)] = m; }
+    Mat6d* mass;  // by body; null: not asked for
+    void operator()(int body, const SpatialInertia<double>& inertia) const {
+      if (mass) mass[body] = inertia.matrix();
+    }
     void operator()(int body, const CompactInertia<double>& inertia) const {
-      inertia.turning.write(mass[idx(body)].bottomRightCorner<3, 3>());
+      if (mass) inertia.turning.write(mass[body].bottomRightCorner<3, 3>());
     }
   };
   const std::vector<Mat6d>& added = terms_->evaluate_added_inertia(t, y + layout_.memory);
   own_.evaluate_inertia(terms_->bodies().data(), terms_->frames().data(),
-                        added.empty() ? nullptr : added.data(), Kept{mass_});
+                        added.empty() ? nullptr : added.data(), Kept{keeps_terms_ ? mass_.data() : nullptr});
 }
 
 void RecursiveSystem::factor(double t, const double* y) {
@@ -149,8 +153,10 @@ void RecursiveSystem::derivative(double t, const double* y, double* ydot) { eval
 
 /// Within a step what drivers prescribe is integrated, as what hangs on it is: at a stage both are off alike,
 /// where their difference would be of a stiff line's. The rates are exact, and project() sets the values.
+SEACRANE_CLONES("avx2")
 void RecursiveSystem::evaluate(double t, const double* y, double* ydot, bool actuators_on_tree) {
   evaluated_at_ = t;
+  keeps_terms_ = loops_.rows() > 0 || !actuators_on_tree;
   followed(t, y);
   place_as_given(y);
   terms_->follow_yaw();
@@ -196,18 +202,18 @@ void RecursiveSystem::solve_acceleration(double* u_rate) {
 }
 
 void RecursiveSystem::solve_with_loops(double* u_rate) {
+  const double *const torque = own_.torque().data(), *const driven = own_.driven_rate().data();
   for (int b = 0; b < model_.body_count(); ++b) {
-    load_[idx(b)] = own_.load(b, terms_->applied(b)).vector();
+    const Wrench<double> load = own_.load(b, terms_->applied(b));
+    articulated_.set_load(b, load);
+    if (keeps_terms_) load_[idx(b)] = load.vector();
   }
-  const auto solve = [&] {
-    articulated_.solve(load_.data(), true, acceleration_.data(), u_rate, own_.torque().data(),
-                       own_.driven_rate().data());
-  };
-  solve();
+  articulated_.solve(true, u_rate, torque, driven);
+  articulated_.write_accelerations(acceleration_.data());
   if (loops_.rows() == 0) return;
   loops_.acceleration_residual(blocks_.data(), acceleration_.data(), residual_);
   loops_.add_load(blocks_.data(), loops_.solve(residual_), load_.data());
-  solve();
+  articulated_.solve(load_.data(), true, acceleration_.data(), u_rate, torque, driven);
 }
 
 /// With what speeds change; where `near` knows which, no others.
@@ -246,7 +252,7 @@ void RecursiveSystem::add_inertial_tensions(double* u_rate) {
     const std::vector<double>& response = force_response_[idx(i)];
     for (std::size_t k = 0; k < forces_.size(); ++k) forces_[k] += tension[i] * response[k];
   }
-  tensions_.add_loads(tension, load_.data());
+  if (keeps_terms_) tensions_.add_loads(tension, load_.data());
   tensions_.add_accelerations(acceleration_);
   for (Eigen::Index i = 0; i < tensions_.count(); ++i) {
     const double pull = tension[i], *const rates = inertial_speed_rates_.col(i).data();
@@ -256,6 +262,12 @@ void RecursiveSystem::add_inertial_tensions(double* u_rate) {
     if (near_[idx(i)].empty()) add(0, tree_.speeds);
     for (const std::size_t c : near_[idx(i)]) add(tree_.clusters[c].u, tree_.clusters[c].speeds);
   }
+}
+
+double RecursiveSystem::condition(double t, const double* y) {
+  std::vector<double> rate(size());
+  evaluate(t, y, rate.data(), false);
+  return std::max(articulated_.condition(mass_.data()), loops_.condition());
 }
 
 /// Of a branch as the tree holds it; of a cut joint and of a driver in rows its multiplier.

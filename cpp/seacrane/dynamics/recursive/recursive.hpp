@@ -65,10 +65,8 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   const BodyTree& tree() const { return tree_; }
   /// Nanoseconds per evaluation by part, each repeated `count` times at (t, y).
   std::vector<std::pair<std::string, double>> time_parts(double t, const double* y, long count);
-  /// How much cancels in the last evaluation: of inertias along the tree, and of the rows that close loops.
-  double condition() const override {
-    return std::max(articulated_.condition(mass_.data()), loops_.condition());
-  }
+  /// How much cancels: of inertias along the tree, and of the rows that close loops.
+  double condition(double t, const double* y);
   Dependence take_dependence() override { return loops_.take_dependence(); }
 
  private:
@@ -108,6 +106,7 @@ class RecursiveSystem final : public Formulation, public PositionMap {
   VecXd kept_multipliers_;
   std::vector<double> forces_;  // see TreeDerivative::read_forces
   Layout layout_;
+  bool keeps_terms_ = false;  // in mass_ and load_, for rows and the Jacobian
   std::vector<Mat6d> mass_;
   std::vector<Vec6d> load_, acceleration_, twist_, direction_;
   std::vector<Wrench<double>> along_;

@@ -27,8 +27,10 @@ struct Strut {
   Vec3d strut_axis;                         // of the universal joint, in the strut frame
   double extension_sign = 1.0, side = 1.0;  // branches of the triangle
   bool slender = false;
-  int element = -1;       // the slide
-  bool slides_up = true;  // its first body is the lower one
+  Vec3d lower_lever, upper_lever;  // of a slender one, ends to the state points of its parts; strut frame
+  bool alike = false;              // both parts of a slender one turn as one
+  int element = -1;                // the slide
+  bool slides_up = true;           // its first body is the lower one
   std::string name;
 };
 
@@ -120,22 +122,32 @@ StrutMotionOf<T> move_strut(const Strut& s, const Mat3<T>& base, const Mat3<T>& 
   return out;
 }
 
-/// The motion of a slender strut. `lower` leads from the parent's state point to the lower end.
+/// That of a slender strut, which turns about the hinge's axis: its own axes along and across the line, and
+/// derivatives of its angle in that of the hinge.
 template <class T>
-StrutMotionOf<T> move_slender_strut(const Strut& s, const Vec3<T>& lower, const Vec3<T>& hinge_lever,
-                                    const Vec3<T>& axis, const Vec3<T>& arm) {
+struct SlenderMotionOf {
+  Vec3<T> along, across;
+  Vec3<T> end, end_rate, end_bend;
+  T turn, turn_bend;
+  T stroke, stroke_rate;
+};
+
+/// `lower` leads from the parent's state point to the lower end.
+template <class T>
+SlenderMotionOf<T> move_slender_strut(const Strut& s, const Vec3<T>& lower, const Vec3<T>& hinge_lever,
+                                      const Vec3<T>& axis, const Vec3<T>& arm) {
   using std::sqrt;
-  StrutMotionOf<T> out;
+  SlenderMotionOf<T> out;
   out.end = hinge_lever + arm;
   out.end_rate = cross<T>(axis, arm);
   out.end_bend = cross<T>(axis, out.end_rate);
   const Vec3<T> d = out.end - lower;
-  const T length = sqrt(d.dot(d)), over_length = T(1) / length;
-  const Vec3<T> along = over_length * d, across = cross<T>(axis, along);
-  const T stretch = along.dot(out.end_rate), turn = over_length * across.dot(out.end_rate);
-  out.turn = turn * axis;
-  out.turn_bend = (over_length * (across.dot(out.end_bend) - T(2) * turn * stretch)) * axis;
-  out.rotation << along, across, axis;
+  const T length = sqrt(dot<T>(d, d)), over_length = T(1) / length;
+  out.along = over_length * d;
+  out.across = cross<T>(axis, out.along);
+  const T stretch = dot<T>(out.along, out.end_rate);
+  out.turn = over_length * dot<T>(out.across, out.end_rate);
+  out.turn_bend = over_length * (dot<T>(out.across, out.end_bend) - T(2) * out.turn * stretch);
   out.stroke = T(s.extension_sign) * length - T(s.offset[2]);
   out.stroke_rate = T(s.extension_sign) * stretch;
   return out;

@@ -45,7 +45,11 @@ inline void TreeKinematics<T>::place_joint(const Cluster& c, const T* q, const T
     Type::Branch::move(c.joint, parent, q, u, motion);
     const Vec3d inwards = -c.joint.child_point;
     const Vec3<T> lever = times<T>(motion.rotation, inwards);
-    place_member<Type::Branch::speeds>(c.members[0], parent, motion, lever, u, bodies[c.body]);
+    if constexpr (requires { Type::Branch::turns_alone; }) {
+      place_hinged(c.members[0], parent, motion, lever, u[0], bodies[c.body]);
+    } else {
+      place_member<Type::Branch::speeds>(c.members[0], parent, motion, lever, u, bodies[c.body]);
+    }
   });
   if (c.struts > 0) place_struts(c, motion, u[0], bodies);
 }
@@ -196,18 +200,29 @@ void ArticulatedTree<T>::factor_cluster(const Cluster& c, Joint& joint) {
   for (int k = 0; k < n; ++k) at_parent[k] = Wrench<T>::zero();
   SpatialInertia<T>& to = bodies_[idx(c.parent)].inertia;
   const bool on_ground = c.parent == ground_;
+  bool any_leaf = false;
+  LeverInertia<T> leaves = LeverInertia<T>::zero();
   for (const Member& m : c.members) {
     const Twist<T>* const column = kinematics_.columns(m);
     const Vec3<T>& reach = kinematics_.over_parent(m.body).reach;
-    bodies_[idx(m.body)].with_inertia([&](const auto& inertia) {
+    const auto weigh = [&](const auto& inertia) {
       for (int k = 0; k < n; ++k) {
         const Wrench<T> weighted = inertia * column[k];
         for (int l = k; l < n; ++l) gram(l, k) += dot(column[l], weighted);
         at_parent[k].add_shifted_from(reach, weighted);
       }
-      if (!on_ground) to.add_shifted_from(reach, inertia);
-    });
+    };
+    const Body& body = bodies_[idx(m.body)];
+    if (body.leaf) {
+      weigh(body.compact);
+      leaves.add(reach, body.compact);
+      any_leaf = true;
+    } else {
+      weigh(body.inertia);
+      if (!on_ground) to.add_shifted_from(reach, body.inertia);
+    }
   }
+  if (!on_ground && any_leaf) to += leaves;
   Mat<n> inverse;
   if constexpr (n > 0) inverse = c.is_driven() ? gram : spd_inverse<n>(gram);
   joint.inverse.template topLeftCorner<n, n>() = inverse;
@@ -223,27 +238,14 @@ void ArticulatedTree<T>::factor_cluster(const Cluster& c, Joint& joint) {
 template <class T>
 template <class Branch>
 void ArticulatedTree<T>::factor_held(const Cluster& c, Joint& joint) {
-  const Body& child = bodies_[idx(c.body)];
-  if (child.leaf) {
-    joint.inverse.template topLeftCorner<3, 3>() = spd_inverse<3>(child.compact.turning.full());
-  } else {
-    joint.free.take(child.inertia);
-  }
+  bodies_[idx(c.body)].with_inertia([&](const auto& inertia) { joint.free.take(inertia); });
   Held& held = joint.held;
   held.on_child = Branch::template held<T>(c.joint, kinematics_.columns(c.members[0]));
   held.on_parent = held.on_child.shifted_from(kinematics_.over_parent(c.body).reach);
-  held.response = response(child, joint, held.on_child);
+  held.response = joint.free.solve(held.on_child);
   held.stiffness = T(1) / dot(held.response, held.on_child);
   if (c.parent == ground_) return;
   bodies_[idx(c.parent)].inertia.subtract_outer(held.on_parent, -(held.stiffness * held.on_parent));
-}
-
-template <class T>
-Twist<T> ArticulatedTree<T>::response(const Body& child, const Joint& joint, const Wrench<T>& wrench) const {
-  if (!child.leaf) return Twist<T>(joint.free.solve(wrench.vector()));
-  const Vec3<T> linear = wrench.force() / child.compact.mass;
-  const Vec3<T> angular = joint.inverse.template topLeftCorner<3, 3>() * wrench.moment();
-  return {linear, angular};
 }
 
 template <class T>
@@ -289,9 +291,9 @@ void ArticulatedTree<T>::gather(const Cluster& c, Joint& joint, bool moving, con
       for (int k = 0; k < 6; ++k) joint.torque[k] = driven ? driven[c.u + k] : T(0);
       return;
     }
-    Vec6<T> sum = -bodies_[idx(c.body)].force.vector();
-    if (torque) sum += Eigen::Map<const Vec6<T>>(torque + c.u);
-    joint.torque = joint.root.coupled < 0 ? joint.free.solve(sum) : sum;
+    Wrench<T> sum = -bodies_[idx(c.body)].force;
+    if (torque) sum += {branch::vector(torque + c.u), branch::vector(torque + c.u + 3)};
+    joint.torque = joint.root.coupled < 0 ? joint.free.solve(sum).vector() : sum.vector();
     return;
   }
   T sum[n + 1];  // one more than none
@@ -326,8 +328,7 @@ void ArticulatedTree<T>::gather(const Cluster& c, Joint& joint, bool moving, con
 template <class T>
 void ArticulatedTree<T>::gather_held(const Cluster& c, Joint& joint, bool moving) {
   const Held& held = joint.held;
-  const Body& child = bodies_[idx(c.body)];
-  const Twist<T> yield = response(child, joint, child.force);
+  const Twist<T> yield = joint.free.solve(bodies_[idx(c.body)].force);
   joint.torque = yield.vector();
   T along = dot(yield, held.on_child);
   if (moving) along += dot(kinematics_.over_parent(c.body).bias, held.on_child);

@@ -81,7 +81,8 @@ class TreeDerivative {
   std::vector<T>& driven_rate() { return driven_rate_; }
 
   /// Inertias of all bodies for the next factor(), and their velocity terms b, eq (5). `frames`: by vessel;
-  /// `added`: what loads add, by body (null: nothing). Calls kept(body, mass), a 6 x 6 or a CompactInertia.
+  /// `added`: what loads add, by body (null: nothing). Calls kept(body, inertia), a SpatialInertia or a
+  /// CompactInertia.
   template <class Kept>
   void evaluate_inertia(const BodyKinematics<T>* bodies, const YawFrame<T>* frames, const Mat6<T>* added,
                         Kept&& kept) {
@@ -95,9 +96,9 @@ class TreeDerivative {
         kept(b, inertia);
         continue;
       }
-      Mat6<T> mass;
-      bias_[idx(b)] = Wrench<T>(full_terms<T>(model_, body, masses_[idx(b)], k, frames, mass));
-      if (added != nullptr) mass += added[b];
+      SpatialInertia<T> mass;
+      bias_[idx(b)] = full_terms<T>(model_, body, masses_[idx(b)], k, frames, mass);
+      if (added != nullptr) mass += SpatialInertia<T>(added[b]);
       articulated_.set_inertia(b, mass);
       kept(b, mass);
     }

@@ -24,6 +24,7 @@ struct Revolute : JointDefaults {
 
   struct Branch : branch::ScalarRates<1> {
     static constexpr int positions = 1, speeds = 1;
+    static constexpr bool turns_alone = true;  // about one direction through the parent's point
     static constexpr const char *position_kinds = "a", *speed_kinds = "a";  // a: rad, l: m
 
     template <class T>

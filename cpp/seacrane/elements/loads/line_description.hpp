@@ -50,7 +50,6 @@ class LineElasticity {
     return T(p.energy) +
            x * (T(p.a[0]) + x * (T(p.a[1] / 2.0) + x * (T(p.a[2] / 3.0) + x * T(p.a[3] / 4.0))));
   }
-  bool is_table() const { return !strains_.empty(); }
 
   static void check(const std::vector<double>& strains, const std::vector<double>& tensions, const Check& c) {
     if (strains.size() != tensions.size() || strains.size() == 1) {

@@ -60,10 +60,10 @@ struct PointForce {
     const auto& k = in.bodies[body];
     const Vec3d total = d.force + view<3>(in.slots + slot);
     Vec3<T> f = total.cast<T>();
-    if (d.body_axes) f = k.rotation * (axes * total).template cast<T>();
-    const Vec3<T> lever = k.rotation * point.cast<T>();
+    if (d.body_axes) f = times<T>(k.rotation, Vec3d(axes * total));
+    const Vec3<T> lever = times<T>(k.rotation, point);
     out.wrench[body].add(f, lever);
-    out.add_power(f.dot(k.velocity + cross<T>(k.angular_velocity, lever)));
+    out.add_power(dot<T>(f, k.velocity + cross<T>(k.angular_velocity, lever)));
   }
 };
 
