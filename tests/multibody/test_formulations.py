@@ -13,9 +13,10 @@ from multibody_runs import CRANK, add_crane, slider_crank, swing_out
 from random_loops import nearly_flat, shape_of
 from random_scenes import Shape, build, moving
 from reference_problems import bricard
+from scipy.spatial.transform import Rotation
 from test_redundant_joints import bars, chain
 
-from seacrane import Model, Run, Scene, SceneError, _core, cases, simulate
+from seacrane import Frame, Model, Run, Scene, SceneError, _core, cases, simulate
 from seacrane.analysis import Evaluator
 from seacrane.arrays import Array
 
@@ -267,3 +268,30 @@ def hanging_chain(links: int, load: float) -> Scene:
 )  # fmt: skip
 def test_auto_takes_the_formulation_that_the_scene_allows(scene: Scene, expected: str) -> None:
     assert Run(scene, t_end=1.0).formulation == expected
+
+
+def test_the_own_axes_of_a_rod_do_not_matter(formulation: str) -> None:
+    """The parts of a cylinder turn as one, or each by a rotation of its own: the same motion either way."""
+
+    def payload(turn: Rotation) -> Array:
+        scene, axes = cases.case2(), turn.as_matrix()
+        rod = scene.bodies["main_rod"]
+        start = Rotation.from_quat(np.roll(rod.quaternion, -1)) * turn
+        scene.replace(
+            "main_rod",
+            kind="body",
+            quaternion=np.roll(start.as_quat(), 1),
+            inertia=axes.T @ rod.inertia @ axes,
+            center_of_mass=axes.T @ rod.center_of_mass,
+        )
+        for joint in list(scene.joints.values()):
+            for side in ("first", "second"):
+                if getattr(joint, side) == "main_rod":
+                    frame = getattr(joint, f"{side}_frame")
+                    own = Frame(point=axes.T @ frame.point, axes=axes.T @ frame.axes)
+                    scene.replace(joint.name, kind="joint", **{f"{side}_frame": own})
+        result = simulate(scene, t_end=10.0, formulation=formulation, rtol=1e-8, dt_out=1.0)
+        return result.select("position", body="payload")
+
+    apart = payload(Rotation.from_euler("xyz", [0.3, -1.1, 2.0])) - payload(Rotation.identity())
+    assert np.abs(apart).max() < 1e-7
